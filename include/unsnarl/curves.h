@@ -150,9 +150,9 @@ class CurveDocument {
   /// writing: of each curve, how it is written if it moved; empty: all smooth.
   std::string patched(std::span<const Curve> curves, bool all_digits = false,
                       std::span<const CurveWriting> writing = {}) const;
-  /// The curves of a file that patched() wrote, flattened as here; along Béziers they may have other points. Throws
-  /// FileError.
-  std::vector<Curve> read_back(const std::string& bytes) const;
+  /// The curves of a file that patched() wrote, flattened as here, or to within this part of that tolerance, (0, 1];
+  /// along Béziers they may have other points. Throws FileError.
+  std::vector<Curve> read_back(const std::string& bytes, double part_of_tolerance = 1) const;
 
  private:
   CurveDocument(CurveFormat format, std::unique_ptr<class CurveFile> file);

@@ -48,6 +48,23 @@ TEST(RerouteCrossings, what_is_left_when_it_is_stopped_crosses_as_before) {
   EXPECT_LT(left, before.crossings.size());
 }
 
+TEST(RerouteCrossings, of_a_line_that_ends_within_a_curve_the_crossing_nearest_to_its_end_is_left) {
+  // A line through both arms of a letter U into a bar that both belong to: it crosses three times, at x = 10, 12
+  // and 20.
+  const Curve letter{
+      .points = {10, 0, 30, 0, 30, 9, 20, 9, 20, 3, 12, 3, 12, 9, 10, 9}, .closed = true, .fixed = {}, .name = {}};
+  for (const double end : {-1.0, 9.0}) {
+    const Curve line{.points = {end, 6, 27, 6}, .closed = false, .fixed = {}, .name = {}};
+    const CrossedCurves before = crossed({letter, line}, 0.1);
+    ASSERT_EQ(before.crossings.size(), 3U);
+    const ReroutedCurves after = reroute_crossings(before, [] { return false; });
+    const std::vector<SegmentPair> left = find_meetings(after.net, before.x);
+    ASSERT_EQ(left.size(), 1U);
+    const double x = before.x(0, after.net.segments[left[0].i][0]);
+    EXPECT_NEAR(x, end < 0 ? 20 : 10, 0.2) << end;
+  }
+}
+
 TEST(RerouteCrossings, the_shortest_parts_are_exchanged_and_pinned_ones_are_not) {
   // A long bar and a small square that reaches into it.
   const Curve bar{.points = {0, 0, 20, 0, 20, 2, 0, 2}, .closed = true, .fixed = {}, .name = {}};

@@ -5,8 +5,13 @@
 #include <map>
 #include <optional>
 
+#include "applications/curves/reversible_sequence.h"
+
 namespace unsnarl {
 namespace {
+
+/// Bends are looked at again whenever this part of a curve's own crossings is opened [E274] (unit: crossings)
+constexpr double part_a_look = 0.125;
 
 /// The waypoints of a curve between two of its crossings, or between a crossing and an end of the curve: from behind
 /// `from` until before `to`, around the end of a closed curve.
@@ -27,11 +32,13 @@ class Rerouting {
       : curves_(curves), stop_(stop), ways_(curves.ways) {}
 
   ReroutedCurves operator()() {
-    while (!stop_()) {
-      for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) turn_all_loops(c);
+    for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) turn_all_loops(c);
+    while (!stop_()) {  // else curves may still cross themselves
       const std::optional<Exchange> next = shortest_exchange();
       if (!next) break;
       exchange(*next);
+      turn_all_loops(next->a.chain);
+      turn_all_loops(next->b.chain);
     }
     for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c)
       if (is_closed(c)) renumber(c);
@@ -66,39 +73,46 @@ class Rerouting {
     for (auto point = way.begin() + begin; point != way.begin() + end; ++point) point->backwards = !point->backwards;
   }
 
-  /// Turns loops of a curve until it does not cross itself.
+  /// Turns loops of a curve until it does not cross itself, first where the strands go on the straightest.
   void turn_all_loops(Index chain) {
-    Way& way = ways_[chain];
-    while (!stop_()) {
-      std::vector<std::ptrdiff_t> first(curves_.crossings.size(), -1);
-      std::ptrdiff_t from = -1, to = -1;
-      double straightest = std::numeric_limits<double>::infinity();
-      for (std::ptrdiff_t k = 0; k < std::ssize(way); ++k) {
-        const Waypoint& point = way[k];
-        if (!point.is_crossing()) continue;
-        std::ptrdiff_t& visit = first[point.crossing];
-        if (visit < 0) {
-          visit = k;
-          continue;
-        }
-        // Both strands meet their own kind: the way in goes on along the other way in, backwards.
-        const double bend = direction(way[visit]).dot(direction(point));
-        if (bend >= straightest) continue;
-        straightest = bend;
-        from = visit;
-        to = k;
+    const Way way = ways_[chain];
+    std::vector<std::pair<Index, Index>> visits;  // of crossings that the curve passes twice
+    std::vector<Index> first(curves_.crossings.size(), -1);
+    for (Index k = 0; k < static_cast<Index>(way.size()); ++k) {
+      if (!way[k].is_crossing()) continue;
+      Index& visit = first[way[k].crossing];
+      if (visit >= 0) visits.emplace_back(visit, k);
+      visit = k;
+    }
+    if (visits.empty()) return;
+    ReversibleSequence sequence(static_cast<Index>(way.size()));
+    // Both strands meet their own kind: the way in goes on along the other way in, backwards.
+    const auto bend = [&](const std::pair<Index, Index>& visit) {
+      const double straight = direction(way[visit.first]).dot(direction(way[visit.second]));
+      return sequence.is_backwards(visit.first) == sequence.is_backwards(visit.second) ? straight : -straight;
+    };
+    while (!visits.empty() && !stop_()) {
+      // Each turn changes the sign of the bend of many; those that are worse now wait for the next look.
+      std::vector<std::pair<double, std::size_t>> by_bend;
+      for (std::size_t k = 0; k < visits.size(); ++k) by_bend.emplace_back(bend(visits[k]), k);
+      std::sort(by_bend.begin(), by_bend.end());
+      auto wanted = static_cast<Index>(part_a_look * static_cast<double>(visits.size())) + 1;
+      for (const auto& [then, k] : by_bend) {
+        if (wanted == 0 || stop_()) break;
+        if (bend(visits[k]) > then) continue;
+        const Index one = sequence.position_of(visits[k].first), other = sequence.position_of(visits[k].second);
+        sequence.reverse(std::min(one, other) + 1, std::abs(one - other) - 1);
+        sequence.remove(visits[k].first);
+        sequence.remove(visits[k].second);
+        visits[k].first = -1;
+        --wanted;
       }
-      if (from < 0) return;
-      // Of a closed curve the part that is passed backwards is the one with fewer points.
-      if (is_closed(chain) && 2 * (to - from) > std::ssize(way)) {
-        std::rotate(way.begin(), way.begin() + to, way.end());
-        from = std::ssize(way) - (to - from);
-        to = from;
-        from = 0;
-      }
-      reverse(way, from + 1, to);
-      way.erase(way.begin() + to);
-      way.erase(way.begin() + from);
+      std::erase_if(visits, [](const auto& visit) { return visit.first < 0; });
+    }
+    ways_[chain].clear();
+    for (const Index k : sequence.order()) {
+      Waypoint& point = ways_[chain].emplace_back(way[k]);
+      point.backwards ^= sequence.is_backwards(k);
     }
   }
 
@@ -157,6 +171,37 @@ class Rerouting {
     return other.length < one.length ? other : one;
   }
 
+  /// Of an open curve and a closed one that cross an odd number of times one crossing stays, whatever is exchanged: the
+  /// one that is nearest to an end of the open curve, which is to be drawn back behind it. One flag a crossing.
+  std::vector<std::uint8_t> crossings_left(const std::vector<Measures>& measures) const {
+    std::vector<Index> closed_curve(curves_.crossings.size(), -1);
+    for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c)
+      for (const Waypoint& point : ways_[c])
+        if (is_closed(c) && point.is_crossing()) closed_curve[point.crossing] = c;
+    std::vector<std::uint8_t> is_left(curves_.crossings.size(), 0);
+    struct Met {
+      Index count = 0, nearest = -1;
+      double length = std::numeric_limits<double>::infinity();
+    };
+    for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) {
+      if (is_closed(c)) continue;
+      std::map<Index, Met> met;  // of each closed curve
+      for (Index k = 0; k < static_cast<Index>(ways_[c].size()); ++k) {
+        const Waypoint& point = ways_[c][k];
+        if (!point.is_crossing() || closed_curve[point.crossing] < 0) continue;
+        Met& with = met[closed_curve[point.crossing]];
+        ++with.count;
+        const double tail = shorter_tail(measures[c], c, k).length;
+        if (tail >= with.length) continue;
+        with.length = tail;
+        with.nearest = point.crossing;
+      }
+      for (const auto& [other, with] : met)
+        if (with.count % 2 == 1 && with.nearest >= 0) is_left[with.nearest] = 1;
+    }
+    return is_left;
+  }
+
   /// The exchange of the shortest parts; none: nothing can be exchanged.
   std::optional<Exchange> shortest_exchange() const {
     std::vector<Measures> measures;
@@ -167,6 +212,7 @@ class Rerouting {
       for (Index k = 0; k < static_cast<Index>(ways_[c].size()); ++k)
         if (ways_[c][k].is_crossing()) places[ways_[c][k].crossing][ways_[c][k].strand] = {c, k};
     }
+    const std::vector<std::uint8_t> is_left = crossings_left(measures);
     std::optional<Exchange> best;
     const auto offer = [&](const Exchange& exchange) {
       if (!(exchange.cost() < (best ? best->cost() : std::numeric_limits<double>::infinity()))) return;
@@ -189,7 +235,7 @@ class Rerouting {
       std::map<Index, std::pair<Index, Index>> seen;  // of each other curve, its first and last crossing so far
       for (Index k = 0; k < static_cast<Index>(ways_[c].size()); ++k) {
         const Waypoint& point = ways_[c][k];
-        if (!point.is_crossing()) continue;
+        if (!point.is_crossing() || is_left[point.crossing] != 0) continue;
         const auto [other, there] = places[point.crossing][1 - point.strand];
         if (const auto [entry, is_first] = seen.emplace(other, std::pair{k, k}); !is_first) {
           offer_arcs(c, entry->second.second, k);

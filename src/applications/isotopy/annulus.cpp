@@ -15,11 +15,15 @@ namespace {
 
 /// Strips of an annulus before it is untangled (unit: strips)
 constexpr int strip_count = 24;
-/// Ranges of the Gaussian, one after the other (unit: mean edges)
+/// Ranges of the Gaussian, one after the other [E276] (unit: mean edges)
 constexpr std::array<double, 3> annulus_ranges = {8, 4, 2};
 constexpr int annulus_iterations = 30;  ///< Iterations with each range, at most (unit: iterations)
 /// Intersections are counted after this many iterations (unit: iterations)
 constexpr int annulus_look_every = 5;
+/// After this many iterations untangling ends unless tangles have become fewer by the share below (unit: iterations)
+constexpr int annulus_trial = 10;
+/// Of the tangles that are there at first, at most so many may be left after the trial [E275] (no unit)
+constexpr double annulus_trial_left = 0.8;
 
 double perimeter(const Points2& p) {
   double length = 0;
@@ -146,7 +150,10 @@ Annuli untangled(const Annuli& annuli, const std::function<bool()>& stop) {
                        if (now.tangles == 0) now.tangles = tangled_strips(now, best.tangles);
                        if (now.tangles < best.tangles) best = std::move(now);
                      }
-                     done = best.tangles == 0 || stop();
+                     const bool is_vain =
+                         range == annulus_ranges.front() && at.iteration == annulus_trial &&
+                         static_cast<double>(best.tangles) > annulus_trial_left * static_cast<double>(annuli.tangles);
+                     done = best.tangles == 0 || is_vain || stop();
                      return done;
                    });
     if (done || best.tangles == before) break;

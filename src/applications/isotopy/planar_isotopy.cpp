@@ -22,7 +22,7 @@ namespace {
 
 /// Points of a curve unless the caller says otherwise, at least (unit: points)
 constexpr int least_points = 200;
-/// Annuli whose rings have more crossings are not untangled (unit: crossings a point of a ring)
+/// Annuli whose rings have more crossings are not untangled [E277] (unit: crossings a point of a ring)
 constexpr double most_tangles_a_point = 0.5;
 /// Curves with more points are not untangled, since an iteration takes too long (unit: points)
 constexpr Index most_points_untangled = 600;

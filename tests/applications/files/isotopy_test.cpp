@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "oracle/crossings_by_brute_force.h"
 
@@ -213,7 +214,13 @@ TEST(PlanarIsotopy, the_animation_has_as_many_drawings_as_frames_there_and_back)
   const Isotopy made = planar_isotopy(std::vector{square(0, 0, 1)}, std::vector{square(1, 0, 2)});
   const std::string text = isotopy_animation_svg(made, 5);
   const std::size_t from = text.find("values=\"") + 8;
-  EXPECT_EQ(std::count(text.begin() + from, text.begin() + text.find('"', from), ';'), 9);
+  const std::string values = text.substr(from, text.find('"', from) - from);
+  EXPECT_EQ(std::count(values.begin(), values.end(), ';'), 9);
+  // All of as many points, so that browsers move from one to the next.
+  EXPECT_NE(text.find("calcMode=\"linear\""), std::string::npos);
+  std::istringstream drawings(values);
+  for (std::string drawing; std::getline(drawings, drawing, ';');)
+    EXPECT_EQ(std::count(drawing.begin(), drawing.end(), ','), 2 * made.points[0]);
 }
 
 TEST(IsotopyFrame, curves_are_simple_as_they_are_read_back_far_from_the_origin_too) {

@@ -110,8 +110,10 @@ std::string CurveDocument::patched(std::span<const Curve> curves, bool all_digit
   return file_->patched(curves, all_digits ? 0 : written_rel * diagonal_of(file_->curves), writing);
 }
 
-std::vector<Curve> CurveDocument::read_back(const std::string& bytes) const {
-  return file_->parse_alike(bytes)->curves;
+std::vector<Curve> CurveDocument::read_back(const std::string& bytes, double part_of_tolerance) const {
+  if (!(part_of_tolerance > 0 && part_of_tolerance <= 1))
+    throw std::invalid_argument(fmt::format("part_of_tolerance is {}; give a number in (0, 1]", part_of_tolerance));
+  return file_->parse_alike(bytes, part_of_tolerance)->curves;
 }
 
 }  // namespace unsnarl

@@ -16,8 +16,8 @@ class CurveFile {
   /// writing: one a curve, or empty, as of CurveDocument::patched.
   virtual std::string patched(std::span<const Curve> moved, double rounding,
                               std::span<const CurveWriting> writing) const = 0;
-  /// Another text of this kind, curves flattened as here.
-  virtual std::unique_ptr<CurveFile> parse_alike(std::string text) const = 0;
+  /// Another text of this kind, curves flattened to within this part of the tolerance here.
+  virtual std::unique_ptr<CurveFile> parse_alike(std::string text, double part_of_tolerance) const = 0;
 
   std::string bytes;
   std::vector<Curve> curves;

@@ -19,6 +19,10 @@ constexpr double joint_apart_rel = 1e-8;
 /// from them, and both are flattened (unit: tolerances of flattening)
 constexpr double most_apart = 10;
 
+/// Béziers that are nearer to each other than their polylines may cross where these don't. So curves are chosen to be
+/// written as Béziers by polylines this much nearer to them (unit: tolerances of flattening)
+constexpr double chosen_part_of_tolerance = 1.0 / 16;
+
 /// Rounds in which curves at fault are written more plainly, before all are (unit: rounds)
 constexpr int most_rounds = 8;
 
@@ -62,13 +66,15 @@ Faults faults_of(const std::vector<Curve>& written, const CurveResult& result) {
   const std::vector<Curve>& curves = result.curves;
   if (written.size() != curves.size()) return {"it has another number of curves", {}};
   Faults faults{{}, std::vector<std::uint8_t>(curves.size(), 0)};
+  double tolerance = 0;
+  for (const Curve& curve : curves) tolerance = std::max(tolerance, curve.tolerance);
   for (std::size_t c = 0; c < written.size(); ++c) {
     const Curve& curve = written[c];
     const bool is_as_long = curve.size() == curves[c].size();
     if (curve.closed != curves[c].closed || (!is_as_long && curve.tolerance == 0))
       return {fmt::format("{} has another number of points", name_of_curve(curve, c)), {}};
     if (curve.tolerance == 0 || curve.points == curves[c].points) continue;
-    if (distance_between(curve, curves[c], result.report.diagonal) <= most_apart * curve.tolerance) continue;
+    if (distance_between(curve, curves[c], result.report.diagonal) <= most_apart * tolerance) continue;
     faults.curves_at_fault[c] = 1;
     faults.text = fmt::format("{} is elsewhere", name_of_curve(curve, c));
   }
@@ -94,9 +100,10 @@ Faults faults_of(const std::vector<Curve>& written, const CurveResult& result) {
   return faults;
 }
 
-Faults faults_of_bytes(const CurveDocument& document, const std::string& bytes, const CurveResult& result) {
+Faults faults_of_bytes(const CurveDocument& document, const std::string& bytes, const CurveResult& result,
+                       double part_of_tolerance) {
   try {
-    return faults_of(document.read_back(bytes), result);
+    return faults_of(document.read_back(bytes, part_of_tolerance), result);
   } catch (const std::invalid_argument& e) {  // a segment that has lost its length
     return {e.what(), {}};
   }
@@ -105,7 +112,7 @@ Faults faults_of_bytes(const CurveDocument& document, const std::string& bytes, 
 }  // namespace
 
 std::string curve_file_faults(const CurveDocument& document, const std::string& bytes, const CurveResult& result) {
-  return faults_of_bytes(document, bytes, result).text;
+  return faults_of_bytes(document, bytes, result, 1).text;
 }
 
 std::string written_curves(const CurveDocument& document, const CurveResult& result) {
@@ -113,7 +120,7 @@ std::string written_curves(const CurveDocument& document, const CurveResult& res
   for (const bool all_digits : {false, true}) {
     for (int round = 0; round < most_rounds; ++round) {
       std::string bytes = document.patched(result.curves, all_digits, writing);
-      const Faults faults = faults_of_bytes(document, bytes, result);
+      const Faults faults = faults_of_bytes(document, bytes, result, chosen_part_of_tolerance);
       if (faults.text.empty()) return bytes;
       bool is_another = false;
       for (std::size_t c = 0; c < faults.curves_at_fault.size(); ++c) {
@@ -121,7 +128,10 @@ std::string written_curves(const CurveDocument& document, const CurveResult& res
         writing[c] = writing[c] == CurveWriting::smooth ? CurveWriting::beziers : CurveWriting::polyline;
         is_another = true;
       }
-      if (!is_another) break;
+      if (is_another) continue;
+      // What is not to be written in another way crossed before.
+      if (curve_file_faults(document, bytes, result).empty()) return bytes;
+      break;
     }
   }
   writing.assign(writing.size(), CurveWriting::polyline);

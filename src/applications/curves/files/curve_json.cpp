@@ -38,7 +38,9 @@ class JsonCurveFile final : public CurveFile {
     }
     return with_edits(bytes, std::move(edits));
   }
-  std::unique_ptr<CurveFile> parse_alike(std::string text) const override { return parse_curve_json(std::move(text)); }
+  std::unique_ptr<CurveFile> parse_alike(std::string text, double /*part_of_tolerance*/) const override {
+    return parse_curve_json(std::move(text));
+  }
 
   std::vector<Place> places;
 };

@@ -33,8 +33,8 @@ class SvgFile final : public CurveFile {
   std::string patched(std::span<const Curve> moved, double rounding,
                       std::span<const CurveWriting> writing) const override;
 
-  std::unique_ptr<CurveFile> parse_alike(std::string text) const override {
-    return parse_svg(std::move(text), 1, flatten);
+  std::unique_ptr<CurveFile> parse_alike(std::string text, double part_of_tolerance) const override {
+    return parse_svg(std::move(text), 1, part_of_tolerance * flatten);
   }
 
   std::vector<SvgShape> shapes;

@@ -71,23 +71,43 @@ std::pair<std::size_t, double> strip_at(const Isotopy& isotopy, double time) {
   return {k, std::clamp((time - from) / (to - from), 0.0, 1.0)};
 }
 
-}  // namespace
-
-std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time) {
-  const auto [k, t] = strip_at(isotopy, time);
+/// The curves in the strip above ring k, at a fraction of its time: a point on each rung.
+std::vector<Curve> cut_of(const Isotopy& isotopy, std::size_t k, double t) {
   const IsotopyRing &from = isotopy.rings[k], &to = isotopy.rings[k + 1];
   std::vector<Curve> curves;
   for (std::size_t c = 0; c < from.curves.size(); ++c) {
     Curve& curve = curves.emplace_back();
     curve.closed = true;
-    if (t == 0 || t == 1) {
-      curve.points = t == 0 ? from.curves[c] : to.curves[c];
-      continue;
-    }
     for (const IsotopyRung& rung : isotopy.rungs[k][c])
       for (int axis = 0; axis < 2; ++axis)
         curve.points.push_back((1 - t) * from.curves[c][2 * rung.lower + axis] +
                                t * to.curves[c][2 * rung.upper + axis]);
+  }
+  return curves;
+}
+
+/// Drawings evenly in time, all of as many points, so that browsers move from one to the next: those of an annulus. Its
+/// first and its last ring have other points than the rings beside them, and look the same.
+std::vector<std::vector<Curve>> drawings_of_annulus(const Isotopy& isotopy, int frames) {
+  const std::size_t last = isotopy.rings.size() - 3;
+  std::vector<std::vector<Curve>> drawings;
+  for (int f = 0; f < frames; ++f) {
+    const auto [k, t] = strip_at(isotopy, static_cast<double>(f) / (frames - 1));
+    drawings.push_back(k < 1 ? cut_of(isotopy, 1, 0) : k > last ? cut_of(isotopy, last, 1) : cut_of(isotopy, k, t));
+  }
+  return drawings;
+}
+
+}  // namespace
+
+std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time) {
+  const auto [k, t] = strip_at(isotopy, time);
+  if (t > 0 && t < 1) return cut_of(isotopy, k, t);
+  std::vector<Curve> curves;
+  for (const std::vector<double>& points : isotopy.rings[t == 0 ? k : k + 1].curves) {
+    Curve& curve = curves.emplace_back();
+    curve.closed = true;
+    curve.points = points;
   }
   return curves;
 }
@@ -100,9 +120,13 @@ std::string isotopy_frame_svg(const Isotopy& isotopy, double time) {
 
 std::string isotopy_animation_svg(const Isotopy& isotopy, int frames) {
   if (frames < 2 || frames > 1000) throw std::invalid_argument(fmt::format("frames is {}; give 2 to 1000", frames));
-  // Drawings have their own numbers of points, so one replaces the other.
+  // Where corners are removed drawings have their own numbers of points, so one replaces the other.
+  const bool is_smooth = isotopy.method != IsotopyMethod::shortening && isotopy.rings.size() >= 4;
   std::vector<std::vector<Curve>> drawings;
-  for (int f = 0; f < frames; ++f) drawings.push_back(isotopy_slice(isotopy, static_cast<double>(f) / (frames - 1)));
+  if (is_smooth)
+    drawings = drawings_of_annulus(isotopy, frames);
+  else
+    for (int f = 0; f < frames; ++f) drawings.push_back(isotopy_slice(isotopy, static_cast<double>(f) / (frames - 1)));
   for (int f = frames - 1; f >= 0; --f) drawings.push_back(drawings[f]);
   std::string text = opening(isotopy);
   for (std::size_t c = 0; c < isotopy.points.size(); ++c) {
@@ -110,9 +134,9 @@ std::string isotopy_animation_svg(const Isotopy& isotopy, int frames) {
     for (const std::vector<Curve>& drawing : drawings)
       values.append(values.empty() ? "" : ";").append(points_text(drawing[c].points));
     text += fmt::format(
-        "<polygon points=\"{}\"><animate attributeName=\"points\" calcMode=\"discrete\" dur=\"{:.6g}s\" "
+        "<polygon points=\"{}\"><animate attributeName=\"points\" calcMode=\"{}\" dur=\"{:.6g}s\" "
         "repeatCount=\"indefinite\" values=\"{}\"/></polygon>\n",
-        points_text(drawings.front()[c].points), 2 * seconds_a_way, values);
+        points_text(drawings.front()[c].points), is_smooth ? "linear" : "discrete", 2 * seconds_a_way, values);
   }
   return text + "</g>\n</svg>\n";
 }
