@@ -28,6 +28,11 @@ constexpr double climb_of_gap = 0.25;
 /// to points (unit: size of the link)
 constexpr double least_nesting_rel = 1e-14;
 
+/// How far a view is turned at first in search of room (unit: tangent of the angle)
+constexpr double first_turn = 0.16;
+/// How far it is turned at last (unit: tangent of the angle)
+constexpr double last_turn = 0.002;
+
 Vec3 point_of(const Link& link, Index component, Index k) {
   const std::vector<double>& p = link.components[component];
   const auto n = static_cast<Index>(p.size() / 3);
@@ -201,6 +206,13 @@ Eigen::Matrix3d frame_along(const Vec3& axis) {
   return frame;
 }
 
+/// The smallest distance that matters at a crossing.
+double room_of(const LinkDiagram& diagram) {
+  double room = std::numeric_limits<double>::infinity();
+  for (const LinkDiagram::Crossing& c : diagram.crossings) room = std::min({room, c.gap, c.radius});
+  return room;
+}
+
 std::vector<Eigen::Matrix3d> views(int count) {
   std::vector<Eigen::Matrix3d> frames(3);
   frames[0] = Eigen::Matrix3d::Identity();
@@ -246,8 +258,7 @@ std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const 
     if (best && stop && stop()) break;
     std::optional<LinkDiagram> diagram = diagram_of(link, frame);
     if (!diagram) continue;
-    double room = std::numeric_limits<double>::infinity();
-    for (const LinkDiagram::Crossing& c : diagram->crossings) room = std::min({room, c.gap, c.radius});
+    const double room = room_of(*diagram);
     const auto key = [](const LinkDiagram& d, double r) {
       return std::tuple(d.connected, d.euler_characteristic(), r);
     };
@@ -256,6 +267,27 @@ std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const 
     best_room = room;
   }
   return best;
+}
+
+LinkDiagram roomier_diagram(const Link& link, LinkDiagram diagram, const std::function<bool()>& stop) {
+  double room = room_of(diagram);
+  for (double turn = first_turn; turn >= last_turn; turn /= 2) {
+    const Eigen::Matrix3d frame = diagram.frame;
+    for (const Vec3& axis : {frame.row(0), frame.row(1)})
+      for (const double sense : {1.0, -1.0}) {
+        if (stop && stop()) return diagram;
+        const Vec3 toward = frame.row(2).transpose() + sense * turn * axis;
+        std::optional<LinkDiagram> turned = diagram_of(link, frame_along(toward.normalized()));
+        if (!turned || turned->connected != diagram.connected ||
+            turned->euler_characteristic() != diagram.euler_characteristic())
+          continue;
+        if (const double its = room_of(*turned); its > room) {
+          room = its;
+          diagram = std::move(*turned);
+        }
+      }
+  }
+  return diagram;
 }
 
 Polynomial alexander_polynomial(const LinkDiagram& diagram) {
