@@ -332,12 +332,7 @@ TEST(SeifertSurface, views_with_hardly_any_room_and_discs_in_one_plane) {
     ASSERT_TRUE(best);
     const LinkDiagram roomier = roomier_diagram(link, *best);
     EXPECT_EQ(roomier.euler_characteristic(), best->euler_characteristic());
-    const auto room = [](const LinkDiagram& d) {
-      double least = 1;
-      for (const LinkDiagram::Crossing& c : d.crossings) least = std::min({least, c.gap, c.radius});
-      return least;
-    };
-    EXPECT_GT(room(roomier), 10 * room(*best));
+    EXPECT_GT(narrowest_nesting(roomier), 2 * narrowest_nesting(*best));
   }
 }
 

@@ -206,13 +206,6 @@ Eigen::Matrix3d frame_along(const Vec3& axis) {
   return frame;
 }
 
-/// The smallest distance that matters at a crossing.
-double room_of(const LinkDiagram& diagram) {
-  double room = std::numeric_limits<double>::infinity();
-  for (const LinkDiagram::Crossing& c : diagram.crossings) room = std::min({room, c.gap, c.radius});
-  return room;
-}
-
 std::vector<Eigen::Matrix3d> views(int count) {
   std::vector<Eigen::Matrix3d> frames(3);
   frames[0] = Eigen::Matrix3d::Identity();
@@ -258,7 +251,8 @@ std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const 
     if (best && stop && stop()) break;
     std::optional<LinkDiagram> diagram = diagram_of(link, frame);
     if (!diagram) continue;
-    const double room = room_of(*diagram);
+    double room = std::numeric_limits<double>::infinity();
+    for (const LinkDiagram::Crossing& c : diagram->crossings) room = std::min({room, c.gap, c.radius});
     const auto key = [](const LinkDiagram& d, double r) {
       return std::tuple(d.connected, d.euler_characteristic(), r);
     };
@@ -269,19 +263,25 @@ std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const 
   return best;
 }
 
+double narrowest_nesting(const LinkDiagram& diagram) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const LinkDiagram::Crossing& c : diagram.crossings) least = std::min(least, std::min(c.gap, c.beside) * c.band);
+  return least;
+}
+
 LinkDiagram roomier_diagram(const Link& link, LinkDiagram diagram, const std::function<bool()>& stop) {
-  double room = room_of(diagram);
+  double room = narrowest_nesting(diagram);
   for (double turn = first_turn; turn >= last_turn; turn /= 2) {
     const Eigen::Matrix3d frame = diagram.frame;
-    for (const Vec3& axis : {frame.row(0), frame.row(1)})
+    for (const int axis : {0, 1})
       for (const double sense : {1.0, -1.0}) {
         if (stop && stop()) return diagram;
-        const Vec3 toward = frame.row(2).transpose() + sense * turn * axis;
+        const Vec3 toward = (frame.row(2) + sense * turn * frame.row(axis)).transpose();
         std::optional<LinkDiagram> turned = diagram_of(link, frame_along(toward.normalized()));
         if (!turned || turned->connected != diagram.connected ||
             turned->euler_characteristic() != diagram.euler_characteristic())
           continue;
-        if (const double its = room_of(*turned); its > room) {
+        if (const double its = narrowest_nesting(*turned); its > room) {
           room = its;
           diagram = std::move(*turned);
         }
