@@ -510,6 +510,23 @@ UNSNARL_EXPORT int unsnarl_knot_isotopy(const unsnarl_curves* start, const unsna
                                         const unsnarl_options* options, unsnarl_context* context,
                                         unsnarl_result** result);
 
+/* Lets a knot repel itself until it comes to rest; every step is proven to be an isotopy, and its length stays
+ * (docs/seifert.md). Of the options it uses `threads` and `time_limit`. Status "time_limit" or "cancelled": stopped; it
+ * is the same knot then too.
+ *
+ * Arrays: "points" (p, 3) float64 and "offsets" (2, 1) int32; p is 200 at least, 2000 at most. Report: "at_rest" (0:
+ * stopped, or no further step could be proven), "energy", "seconds". */
+UNSNARL_EXPORT int unsnarl_relaxed_wire(const unsnarl_curves* knot, const unsnarl_options* options,
+                                        unsnarl_context* context, unsnarl_result** result);
+
+/* A tube around each component of a link, which does not run through itself and meets a surface of triangles that spans
+ * the link in one connected set of pairs of faces a component.
+ *
+ * Arrays: "positions" (n, 3) float64 and "corners" (m, 3) int32. Report: "radius"; 0: no tube of some radii down to 5
+ * millionths of the diagonal does, and the arrays are empty. */
+UNSNARL_EXPORT int unsnarl_knot_tube(const unsnarl_curves* link, const unsnarl_surface* spanning,
+                                     unsnarl_result** result);
+
 /* A knot or link by its name: "3_1" to "10_165" as in Rolfsen's table, "hopf", "borromean", "circle", "goeritz", ...
  * Arrays "points" (p, 3) float64 and "offsets" (curves + 1, 1) int32 as in unsnarl_curves. */
 UNSNARL_EXPORT int unsnarl_knot_of_table(const char* name, unsnarl_result** result);

@@ -45,6 +45,25 @@ def test_a_surface_that_is_brought_is_untangled():
         unsnarl.untangled_seifert_surface(positions, [[0, 1, 2], [0, 1, 3]])
 
 
+def test_a_relaxed_wire_is_spanned_and_shown_by_a_tube():
+    knot = unsnarl.knot_of_table("kinks_1")
+    wire = unsnarl.relaxed_wire(knot)
+    assert wire.status == "embedded" and wire.report["at_rest"] and len(wire.points) >= 200
+    spread = np.linalg.norm(wire.points - wire.points.mean(axis=0), axis=1)
+    assert spread.max() < 1.05 * spread.min()  # an unknot comes to rest as a circle
+    surface = unsnarl.seifert_surface(wire.points, fair=False)
+    assert surface.report["hold"] and surface.report["genus"] == 0
+    tube = unsnarl.knot_tube(wire.points, surface.positions, surface.faces)
+    assert tube.radius > 0 and len(unsnarl.find_intersections(tube.positions, tube.faces)) == 0
+    distances = np.linalg.norm(tube.positions[:, None] - wire.points[None], axis=2).min(axis=1)
+    assert tube.radius * 0.99 < distances.min() and distances.max() < 2 * tube.radius
+    # Where the surface's own corners are elsewhere, a tube around the link does not meet it: there is none.
+    assert unsnarl.knot_tube(wire.points, surface.positions + 100, surface.faces).radius == 0
+    assert unsnarl.relaxed_wire(knot, time_limit=1e-9).status == "time_limit"
+    with pytest.raises(ValueError, match="component"):
+        unsnarl.relaxed_wire(unsnarl.knot_of_table("hopf"))
+
+
 def test_a_square_becomes_an_l():
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
     ell = np.array([[0, 0], [5, 0], [5, 1], [1, 1], [1, 5], [0, 5]])

@@ -118,6 +118,53 @@ def _findings(outcome: Outcome) -> dict[str, Any]:
     return report
 
 
+@dataclass(frozen=True)
+class KnotTube:
+    """What knot_tube gives back."""
+
+    positions: NDArray[np.float64]
+    """(n, 3); empty where there is no tube."""
+    faces: NDArray[np.int32]
+    """(m, 3) triangles."""
+    radius: float
+    """0: no tube was found."""
+
+
+def knot_tube(link: Any, positions: Any, faces: Any) -> KnotTube:
+    """A tube around each component of a link, to show it with a surface that spans it.
+
+    Takes the link as seifert_surface does, and positions (n, 3) and faces (m, 3) of the surface. The tube does not run
+    through itself, and along each component it meets the surface in one band of faces, by exact arithmetic. Its radius
+    is 2 % of the diagonal of the link's bounding box, or less if needed, down to 5 millionths of it.
+    """
+    polygons = polylines_of(link, 3, "component")
+    made = call("knot_tube", polygons.struct(), surface_of(positions, faces).struct())
+    return KnotTube(made.array("positions"), made.array("corners"), made.report["radius"])
+
+
+@dataclass(frozen=True)
+class RelaxedWire:
+    """What relaxed_wire gives back."""
+
+    points: NDArray[np.float64]
+    """(n, 3) of the knot, 200 at least."""
+    status: Status
+    """embedded; time_limit, cancelled: stopped. It is the same knot then too."""
+    report: dict[str, Any]
+    """"at_rest": False where it was stopped or no further step could be proven; its "energy"; "seconds"."""
+
+
+def relaxed_wire(knot: Any, *, time_limit: float = 0, progress: OnProgress = None) -> RelaxedWire:
+    """Lets a knot repel itself until it comes to rest. Every step is proven to be an isotopy; its length stays.
+
+    Takes an array (n, 3) of at most 2,000 points, or a list of one, the seconds after which to stop (0: none), and
+    progress as seifert_surface does. Raises ValueError for what is no knot.
+    """
+    polygon = polylines_of(knot, 3, "component")
+    made = call_and_wait("relaxed_wire", polygon.struct(), options_of(time_limit=time_limit), progress=progress)
+    return RelaxedWire(made.polylines()[0], made.status, made.report)
+
+
 def knot_of_table(name: str) -> list[NDArray[np.float64]]:
     """The points (n, 3) of each component of a knot or link: "3_1" to "10_165" as in Rolfsen's table, "hopf",
     "whitehead", "borromean", "t_2_4", "t_2_4_reversed", "t_3_7", "unknot"; diagrams of the unknot: "circle", "kinks_1"

@@ -31,6 +31,7 @@ enum class Work : unsigned {
   isotopy = 1 << 7,
   routes = 1 << 8,
   knot_isotopy = 1 << 9,
+  relaxed_wire = 1 << 10,
 };
 
 /// What the caller's struct says, and defaults for fields that it does not have yet. NULL: the defaults. Throws where

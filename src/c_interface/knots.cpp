@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "arguments.h"
 #include "results.h"
 #include "unsnarl/knot_isotopy.h"
@@ -28,6 +30,15 @@ unsnarl_result moved(const Link& start, const Link& end, const unsnarl_options& 
   return result;
 }
 
+unsnarl_result relaxed(const Link& knot, const unsnarl_options& given, Context* context) {
+  const RelaxedWire wire = relaxed_wire(knot, given.time_limit, context);
+  unsnarl_result result;
+  result.status = to_string(wire.status);
+  result.report = Json{{"at_rest", wire.at_rest}, {"energy", wire.energy}, {"seconds", wire.seconds}}.dump();
+  add_polylines(result, wire.link.components, 3);
+  return result;
+}
+
 }  // namespace
 }  // namespace unsnarl::c_interface
 
@@ -39,5 +50,12 @@ int unsnarl_knot_isotopy(const unsnarl_curves* start, const unsnarl_curves* end,
   return hand_out(result, [&] {
     return moved(link_of(curves_of(start, "start")), link_of(curves_of(end, "end")),
                  options_of(options, Work::knot_isotopy), context_of(context));
+  });
+}
+
+int unsnarl_relaxed_wire(const unsnarl_curves* knot, const unsnarl_options* options, unsnarl_context* context,
+                         unsnarl_result** result) {
+  return hand_out(result, [&] {
+    return relaxed(link_of(curves_of(knot, "knot")), options_of(options, Work::relaxed_wire), context_of(context));
   });
 }

@@ -102,6 +102,18 @@ int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_
   });
 }
 
+int unsnarl_knot_tube(const unsnarl_curves* link, const unsnarl_surface* spanning, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    const SurfaceView view = view_of(surface_of(spanning));
+    check_corners(view);
+    KnotTube tube = knot_tube(link_of(curves_of(link, "link")), view);
+    unsnarl_result made;
+    made.report = Json{{"radius", tube.radius}}.dump();
+    add_triangles(made, std::move(tube.surface));
+    return made;
+  });
+}
+
 int unsnarl_knot_of_table(const char* name, unsnarl_result** result) {
   return hand_out(result, [&] {
     require(name, "name");

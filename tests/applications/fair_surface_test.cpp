@@ -56,20 +56,17 @@ int folds(const SpanningMesh& mesh) {
   return count;
 }
 
-TEST(Fair, the_curvature_term_unfolds) {
-  int with = 0, without = 0;
-  for (const char* name : {"borromean", "8_18", "9_40", "10_123"}) {
+TEST(Fair, bends_are_smoothed) {
+  for (const char* name : {"3_1", "5_2", "6_2"}) {
+    SCOPED_TRACE(name);
     const Link link = knot_of_table(name);
     const SpanningMesh start = spanning_start(link, *best_diagram(link, 60), 0.2);
-    const auto faired = [&](double curvature) {
+    const auto faired = [&](double bending) {
       return fair(
-          start, static_cast<Index>(link.point_count()), 0.2, {.curvature = curvature}, [](double) {},
-          [] { return true; });
+          start, static_cast<Index>(link.point_count()), 0.2, {.bending = bending}, [](double) {}, [] { return true; });
     };
-    with += folds(faired(FairOptions().curvature));
-    without += folds(faired(0));
+    EXPECT_LT(folds(faired(FairOptions().bending)), folds(faired(0)));
   }
-  EXPECT_LT(with, without);
 }
 
 TEST(Fair, boundaries_stay_and_minimal_surfaces_are_found) {
@@ -79,7 +76,8 @@ TEST(Fair, boundaries_stay_and_minimal_surfaces_are_found) {
       near, 2 * around, 0.1, {}, [](double) {}, [] { return true; });
   for (Index v = 0; v < 2 * around; ++v) EXPECT_EQ(mesh.x[v], near.x[v]);
   // The catenoid r = c cosh(z / c) through r = 1 at z = 0.3 is 0.953 wide at its waist.
-  EXPECT_NEAR(thinnest(mesh), 0.953, 0.01);
+  // Bends make it a little wider.
+  EXPECT_NEAR(thinnest(mesh), 0.953, 0.015);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "applications/seifert/link_diagram.h"
+#include "applications/seifert/seifert_matrix.h"
 #include "geometry/splitmix.h"
 #include "unsnarl/document.h"
 #include "unsnarl/intersections.h"
@@ -233,6 +234,28 @@ TEST(UntangledSeifertSurface, refuses_what_spans_no_link) {
   EXPECT_THROW(untangled_seifert_surface(naive_strip(), {.handles = 1}), std::invalid_argument);
 }
 
+/// Two flat rings one above the other, whose middles cross at two places when seen from above. At one of them,
+/// triangles are so large that push-offs of the two sides would pass each other.
+TEST(SeifertMatrix, push_offs_of_sheets_that_face_each_other_keep_their_order) {
+  constexpr int fine = 40, coarse = 4, n = fine + coarse;
+  std::vector<Vec3> x;
+  std::vector<Triangle> faces;
+  for (const Vec3& middle : {Vec3(0, 0, 0), Vec3(0.3, 0, 5e-4)}) {
+    const auto first = static_cast<Index>(x.size());
+    for (int k = 0; k < n; ++k) {
+      const double part = k < fine ? static_cast<double>(k) / fine : 1 + static_cast<double>(k - fine) / coarse;
+      const double angle = std::numbers::pi * part;
+      for (const double radius : {1.0, 2.0}) x.push_back(middle + radius * Vec3(std::cos(angle), std::sin(angle), 0));
+      const Index a = first + 2 * k, b = first + 2 * ((k + 1) % n);
+      faces.push_back({a, a + 1, b + 1});
+      faces.push_back({a, b + 1, b});
+    }
+  }
+  const SeifertMatrix matrix = seifert_matrix(x, faces);
+  EXPECT_EQ(matrix.size, 2);
+  EXPECT_EQ(matrix.entries, std::vector<std::int64_t>(4, 0));
+}
+
 TEST(SeifertSurface, as_built_it_is_embedded_whatever_the_knot) {
   for (const char* name : {"5_2", "8_19", "10_139", "10_165", "borromean", "t_3_7"}) {
     SCOPED_TRACE(name);
@@ -279,6 +302,38 @@ TEST(SeifertSurface, flat_and_steep_knots_and_planar_diagrams_are_spanned) {
   Link flat = knot_of_table("4_1");
   for (std::size_t k = 2; k < flat.components[0].size(); k += 3) flat.components[0][k] *= 1e-14;
   EXPECT_THROW(spanned(flat, {.fair = false}), std::invalid_argument);
+}
+
+/// In its simplest view, three strands of the first polygon cross in nearly one place. That of the second one is along
+/// an axis, so that discs lie in a plane of coordinates, and some look to either side of it.
+TEST(SeifertSurface, views_with_hardly_any_room_and_discs_in_one_plane) {
+  const char* const narrow =
+      "0.079 0.3751 0.4632\n0.4696 0.3638 0.2488\n0.8365 0.0654 0.5435\n0.0736 0.6108 0.4492\n"
+      "0.6419 0.0955 0.7244\n0.1861 0.5414 0.2741\n0.4044 0.9466 0.3314\n0.0732 0.3075 0.1709\n"
+      "0.3371 0.8289 0.9036\n0.0412 0.3892 0.743\n0.9884 0.3171 0.4345\n0.2653 0.6549 0.2571\n"
+      "0.1804 0.7665 0.6691\n0.6113 0.2233 0.1244\n0.9999 0.9705 0.2714\n0.9763 0.8184 0.8327\n"
+      "0.9135 0.0357 0.196\n0.8878 0.684 0.3722\n0.6284 0.3222 0.4356\n0.4498 0.4647 0.9781\n"
+      "0.891 0.027 0.2004\n0.1163 0.2701 0.6535\n0.245 0.9584 0.43\n0.7965 0.0572 0.9983\n"
+      "0.5377 0.2768 0.2226\n0.2394 0.7096 0.0301\n0.261 0.6357 0.2707\n0.4838 0.2416 0.7205\n";
+  const char* const level =
+      "0.915 0.853 0.669\n0.324 0.722 0.94\n0.913 0.568 0.89\n0.892 0.303 0.561\n0.643 0.451 0.354\n"
+      "0.038 0.206 0.467\n0.003 0.631 0.166\n0.447 0.592 0.786\n0.235 0.011 0.375\n0.357 0.811 0.314\n"
+      "0.062 0.532 0.375\n0.429 0.159 0.575\n0.464 0.05 0.999\n0.241 0.131 0.604\n0.164 0.961 0.15\n"
+      "0.556 0.035 0.604\n0.841 0.42 0.006\n0.965 0.14 0.219\n0.201 0.889 0.876\n0.454 0.281 0.329\n"
+      "0.45 0.137 0.667\n0.291 0.383 0.463\n0.882 0.407 0.182\n0.213 0.748 0.599\n0.269 0.825 0.767\n"
+      "0.212 0.016 0.411\n0.423 0.88 0.567\n0.396 0.106 0.832\n0.59 0.42 0.252\n0.54 0.406 0.621\n"
+      "0.192 0.818 0.726\n0.055 0.221 0.96\n0.223 0.036 0.639\n0.782 0.958 0.921\n0.869 0.393 0.766\n"
+      "0.579 0.612 0.239\n0.43 0.983 0.686\n0.234 0.061 0.239\n0.646 0.019 0.535\n0.061 0.82 0.06\n"
+      "0.191 0.147 0.813\n0.156 0.047 0.517\n0.265 0.363 0.586\n0.067 0.397 0.075\n";
+  for (const char* polygon : {narrow, level}) {
+    const Link link = parse_link(polygon);
+    EXPECT_TRUE(spanned(link, {.fair = false}).hold());
+    const std::optional<LinkDiagram> best = best_diagram(link, 60);
+    ASSERT_TRUE(best);
+    const LinkDiagram roomier = roomier_diagram(link, *best);
+    EXPECT_EQ(roomier.euler_characteristic(), best->euler_characteristic());
+    EXPECT_GT(narrowest_nesting(roomier), 2 * narrowest_nesting(*best));
+  }
 }
 
 TEST(SeifertSurface, nearly_flat_polygons_are_spanned_though_the_best_view_is_from_their_side) {

@@ -195,7 +195,7 @@ double EmbeddedMesh::soundness_of(const Triangle& t) const {
   return longest > 0 ? area / longest / thin : -1;
 }
 
-double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b, double gap) const {
+double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b, double gap, double below) const {
   const auto points = [&](const Triangle& t) { return TrianglePoints{x_[t[0]], x_[t[1]], x_[t[2]]}; };
   std::array<int, 3> shared{};
   int count = 0;
@@ -205,7 +205,7 @@ double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b, dou
   if (count == 0) {
     const TrianglePoints p = points(a), q = points(b);
     const double wanted = std::min(gap, gap_of_edge * std::min(shortest_edge(p), shortest_edge(q)));
-    if (are_separated(p, q, wanted)) return 1;
+    if (are_separated(p, q, std::max(below, 0.0) * wanted)) return 1;
     if (triangles_meet(p, q) != Meeting::no) return -1;
     return wanted > 0 ? std::sqrt(squared_distance(p, q)) / wanted : 1;
   }
@@ -237,7 +237,7 @@ double EmbeddedMesh::clearance(std::span<const Triangle> faces, std::span<const 
   for (std::size_t i = 0; i < faces.size() && result > enough; ++i) {
     const Triangle& t = faces[i];
     for (std::size_t j = i + 1; j < faces.size() && result > enough; ++j)
-      result = std::min(result, soundness_of_pair(t, faces[j], gap));
+      result = std::min(result, soundness_of_pair(t, faces[j], gap, result));
     const double reach = std::min(gap, gap_of_edge * shortest_edge({x_[t[0]], x_[t[1]], x_[t[2]]}));
     const Vec3 lo = (x_[t[0]].cwiseMin(x_[t[1]]).cwiseMin(x_[t[2]]).array() - reach).matrix();
     const Vec3 hi = (x_[t[0]].cwiseMax(x_[t[1]]).cwiseMax(x_[t[2]]).array() + reach).matrix();
@@ -247,7 +247,7 @@ double EmbeddedMesh::clearance(std::span<const Triangle> faces, std::span<const 
       const Vec3 &a = x_[other[0]], &b = x_[other[1]], &c = x_[other[2]];
       for (int k = 0; k < 3; ++k)
         if (std::min({a[k], b[k], c[k]}) > hi[k] || std::max({a[k], b[k], c[k]}) < lo[k]) return;
-      result = std::min(result, soundness_of_pair(t, other, gap));
+      result = std::min(result, soundness_of_pair(t, other, gap, result));
     });
   }
   for (const Index f : without) is_without_[f] = 0;

@@ -64,6 +64,8 @@ class EmbeddedMesh {
   /// Only this many vertices can be moved or removed: all but the boundary's, which come first.
   Index boundary_count() const { return boundary_count_; }
   Index vertex_count() const { return static_cast<Index>(x_.size()); }
+  /// -1: where the boundary is.
+  std::array<Index, 2> faces_at(const Edge& edge) const;
   bool is_alive(Index v) const { return !faces_of_[v].empty(); }
   const Vec3& position(Index v) const { return x_[v]; }
   std::span<const Index> faces_of(Index v) const { return faces_of_[v]; }
@@ -85,7 +87,6 @@ class EmbeddedMesh {
   SpanningMesh compact() const;
 
  private:
-  std::array<Index, 2> faces_at(const Edge& edge) const;
   std::vector<Index> neighbours(Index v) const;
   Vec3 normal(const Triangle& t) const;  // not of unit length
   /// How far the thinnest of the faces is from being too thin: 0: no area; 1: none is thin.
@@ -98,7 +99,8 @@ class EmbeddedMesh {
   /// `before` (faces `old`) was no better.
   bool is_improved(std::span<const Triangle> before, std::span<const Triangle> after, std::span<const Index> old,
                    Index v, const Vec3& to);
-  double soundness_of_pair(const Triangle& a, const Triangle& b, double gap) const;
+  /// below: what is no less than this may be given back as 1.
+  double soundness_of_pair(const Triangle& a, const Triangle& b, double gap, double below) const;
   double squared_longest_edge(const Triangle& t) const;
   double soundness_of(const Triangle& t) const;
   void erase(Index face);

@@ -72,33 +72,42 @@ double cotangent(const Vec3& corner, const Vec3& a, const Vec3& b) {
   return u.dot(v) / std::max(u.cross(v).norm(), least_sine * u.norm() * v.norm());
 }
 
-/// From a vertex to the middle of its neighbours: where edges are equally long, half a squared edge times the mean
-/// curvature, along the normal.
-struct Umbrella {
+/// The bend at an edge ab between faces with third corners c and d is c + d - a - b: where triangles are equilateral,
+/// as long as their height times the angle between them. The sum of its squares over edges around a vertex is least
+/// where the vertex goes by arrow / count (the quadratic bending energy of M. Bergou, M. Wardetzky, D. Harmon, D. Zorin
+/// and E. Grinspun, "A Quadratic Bending Model for Inextensible Surfaces", 2006, for equal triangles).
+struct Bends {
   Vec3 arrow = Vec3::Zero();
-  double share = 0;  ///< one by the number of neighbours
+  double count = 0;  ///< edges
 };
 
-Umbrella umbrella(const EmbeddedMesh& mesh, Index v) {
-  Umbrella u;
-  // Inside the surface, every neighbour is in two faces.
-  for (const Index f : mesh.faces_of(v))
-    for (const Index w : mesh.face(f))
-      if (w != v) u.arrow += 0.5 * (mesh.position(w) - mesh.position(v));
-  u.share = 1.0 / static_cast<double>(mesh.faces_of(v).size());
-  u.arrow *= u.share;
-  return u;
+/// Of all edges inside the surface that end at the vertex or lie opposite to it, those at the boundary's vertices too.
+Bends bends_around(const EmbeddedMesh& mesh, Index v) {
+  Bends bends;
+  const Vec3 p = mesh.position(v);
+  // Inside the surface, every edge that ends at the vertex is in two faces.
+  for (const Index f : mesh.faces_of(v)) {
+    const Triangle& t = mesh.face(f);
+    const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+    const Index a = t[(k + 1) % 3], b = t[(k + 2) % 3];
+    const Vec3 ends = mesh.position(a) + mesh.position(b);
+    bends.arrow += 0.5 * ends - p;
+    bends.count += 1;
+    const std::array<Index, 2> beside = mesh.faces_at({a, b});
+    if (beside[1] < 0) continue;
+    for (const Index w : mesh.face(beside[0] == f ? beside[1] : beside[0]))
+      if (w != a && w != b) bends.arrow += ends - p - mesh.position(w);
+    bends.count += 1;
+  }
+  return bends;
 }
 
-/// The target of a vertex: along the normal the place where area and curvature around it are least, along the surface
-/// the middle of its neighbours.
+/// The target of a vertex: along the normal the place where area and bends around it are least, along the surface the
+/// middle of its neighbours.
 Vec3 wanted(const EmbeddedMesh& mesh, Index v, const FairOptions& options) {
   const Vec3 p = mesh.position(v);
   Vec3 normal = Vec3::Zero(), pull = Vec3::Zero(), middle = Vec3::Zero();
   double weights = 0, areas = 0;
-  const Umbrella own = umbrella(mesh, v);
-  Vec3 others = Vec3::Zero();
-  double squared_shares = 1;
   for (const Index f : mesh.faces_of(v)) {
     const Triangle& t = mesh.face(f);
     const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
@@ -113,19 +122,13 @@ Vec3 wanted(const EmbeddedMesh& mesh, Index v, const FairOptions& options) {
       pull += w * (end - p);
       weights += w;
     }
-    // The neighbours in their order: each is the next corner of one face.
-    if (const Index w = t[(k + 1) % 3]; w >= mesh.boundary_count()) {
-      const Umbrella u = umbrella(mesh, w);
-      others += u.share * u.arrow;
-      squared_shares += u.share * u.share;
-    }
   }
   if (!(areas > 0) || !(weights > 0)) return p;
   const double norm = normal.norm();
   const Vec3 n = norm > 0 ? Vec3(normal / norm) : Vec3(Vec3::Zero());
   const Vec3 along = middle / areas - p;
-  const double curvature = 2 * options.curvature;
-  const Vec3 across = (pull / weights + curvature * (own.arrow - others)) / (1 + curvature * squared_shares);
+  const Bends bends = bends_around(mesh, v);
+  const Vec3 across = (pull / weights + options.bending * bends.arrow) / (1 + options.bending * bends.count);
   if (norm < folded_below * areas) return p + across;
   return p + options.over_relaxation * across.dot(n) * n + (along - along.dot(n) * n);
 }

@@ -17,16 +17,15 @@ struct FairOptions {
   /// A step goes this far toward the minimum along a vertex's own way, beyond it as in successive over-relaxation; more
   /// lets coarse meshes oscillate (no unit)
   double over_relaxation = 1.4;
-  /// Weight of the curvature, the integral of H^2 times a squared edge of the level, against the area. H is taken with
-  /// the metric held, so that vertices move by a linear equation [E201] (no unit)
-  double curvature = 2;
+  /// Weight of the bends at edges against the area, where triangles are equilateral [E278] (no unit)
+  double bending = 3;
   /// Gap to keep between sheets, wide enough that a picture shows two (unit: edge length of the level)
   double gap_of_edge = 0.3;
 };
 
 /// Shrinks the area of an embedded surface with fixed boundary, remeshing to triangles of about this edge length, and
 /// keeps it embedded in every step: vertices go to where the area of the triangles around them (the mean curvature flow
-/// of U. Pinkall and K. Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993) and the curvature
+/// of U. Pinkall and K. Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993) and the bends
 /// are least, and along the surface to the middle of their neighbours. Sheets that meet stay apart by a gap.
 /// `progress`: called once a sweep with the part that is done, in [0, 1]. `goes_on`: asked all the time; false: stop.
 SpanningMesh fair(SpanningMesh mesh, Index boundary_count, double edge, const FairOptions& options,

@@ -28,6 +28,11 @@ constexpr double climb_of_gap = 0.25;
 /// to points (unit: size of the link)
 constexpr double least_nesting_rel = 1e-14;
 
+/// How far a view is turned at first in search of room (unit: tangent of the angle)
+constexpr double first_turn = 0.16;
+/// How far it is turned at last (unit: tangent of the angle)
+constexpr double last_turn = 0.002;
+
 Vec3 point_of(const Link& link, Index component, Index k) {
   const std::vector<double>& p = link.components[component];
   const auto n = static_cast<Index>(p.size() / 3);
@@ -256,6 +261,33 @@ std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const 
     best_room = room;
   }
   return best;
+}
+
+double narrowest_nesting(const LinkDiagram& diagram) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const LinkDiagram::Crossing& c : diagram.crossings) least = std::min(least, std::min(c.gap, c.beside) * c.band);
+  return least;
+}
+
+LinkDiagram roomier_diagram(const Link& link, LinkDiagram diagram, const std::function<bool()>& stop) {
+  double room = narrowest_nesting(diagram);
+  for (double turn = first_turn; turn >= last_turn; turn /= 2) {
+    const Eigen::Matrix3d frame = diagram.frame;
+    for (const int axis : {0, 1})
+      for (const double sense : {1.0, -1.0}) {
+        if (stop && stop()) return diagram;
+        const Vec3 toward = (frame.row(2) + sense * turn * frame.row(axis)).transpose();
+        std::optional<LinkDiagram> turned = diagram_of(link, frame_along(toward.normalized()));
+        if (!turned || turned->connected != diagram.connected ||
+            turned->euler_characteristic() != diagram.euler_characteristic())
+          continue;
+        if (const double its = narrowest_nesting(*turned); its > room) {
+          room = its;
+          diagram = std::move(*turned);
+        }
+      }
+  }
+  return diagram;
 }
 
 Polynomial alexander_polynomial(const LinkDiagram& diagram) {

@@ -55,6 +55,13 @@ std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& f
 /// after each view; true: the best of those seen is enough, once there is one.
 std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const std::function<bool()>& stop = {});
 
+/// Room for windings of the surface around an edge, at the narrowest crossing: width times length, an area.
+double narrowest_nesting(const LinkDiagram& diagram);
+
+/// Of this view and some near it that are as simple, the one with largest narrowest_nesting(): views are turned by
+/// smaller and smaller angles.
+LinkDiagram roomier_diagram(const Link& link, LinkDiagram diagram, const std::function<bool()>& stop = {});
+
 /// The Alexander polynomial, all variables equal, by Fox calculus on the Wirtinger presentation; without units.
 Polynomial alexander_polynomial(const LinkDiagram& diagram);
 

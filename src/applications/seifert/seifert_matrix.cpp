@@ -146,7 +146,8 @@ class PushOffs {
  private:
   std::optional<std::array<Polygon, 2>> push_so_far(const Loop& loop, double limit_rel, double times) {
     const double limit = limit_rel * size_;
-    const auto offset = [&](Index f) { return times * std::min(offset_of_height * room(f), limit); };
+    // Another one for each face: faces in one plane, as discs are, may look to either side of it.
+    const auto offset = [&](Index f) { return times * jitter(f) * std::min(offset_of_height * room(f), limit); };
     std::array<Polygon, 2> sides;
     const std::size_t n = loop.faces.size();
     for (std::size_t k = 0; k < n; ++k) {

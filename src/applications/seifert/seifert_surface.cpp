@@ -118,15 +118,16 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
   check_link(link);
   RunControl control(context, {.time_s = options.time_limit_s});
   SeifertResult result;
-  const std::optional<LinkDiagram> diagram = best_diagram(link, options.views, [&] { return control.stopped(); });
-  if (!diagram)
-    throw std::invalid_argument("no view of the link tells its strands apart; are some closer than rounding?");
-  result.crossings = diagram->crossings.size();
-  result.circles = static_cast<std::size_t>(diagram->circles);
+  const auto stop = [&] { return control.stopped(); };
+  std::optional<LinkDiagram> best = best_diagram(link, options.views, stop);
+  if (!best) throw std::invalid_argument("no view of the link tells its strands apart; are some closer than rounding?");
+  const LinkDiagram diagram = roomier_diagram(link, std::move(*best), stop);
+  result.crossings = diagram.crossings.size();
+  result.circles = static_cast<std::size_t>(diagram.circles);
   const double edge = edge_length(link, options);
   SpanningMesh start;
   try {
-    start = spanning_start(link, *diagram, disc_step * edge, options.handles);
+    start = spanning_start(link, diagram, disc_step * edge, options.handles);
   } catch (const NoSpanningStart& e) {
     return without_surface(std::move(result), e.what());
   }
