@@ -23,7 +23,7 @@ MORE = {
     "sweep": ["in.obj"],
     "tetgen": ["in.obj"],
 }
-WITHOUT_PROGRAM = {"ablations", "build_packages", "build_wheel", "compare", "peers", "release"}
+WITHOUT_PROGRAM = {"ablations", "build_packages", "build_wheel", "compare", "paper_figures", "peers", "release"}
 # Names that scripts give to what they write, and some that they have no business with.
 CONTENT = ["in.obj", "thesis.txt", "results.csv", "report.json", "fixed.obj", "out.json", "meshes/a.obj", "work/1/a.obj",
            "worst/a.png", "undisturbed/a", "killed/a", "parts/a", "samples/a.obj", ".hidden/a"]
