@@ -150,8 +150,8 @@ class CurveDocument {
   /// writing: of each curve, how it is written if it moved; empty: all smooth.
   std::string patched(std::span<const Curve> curves, bool all_digits = false,
                       std::span<const CurveWriting> writing = {}) const;
-  /// The curves of a file that patched() wrote, flattened as here, or to within this part of that tolerance, (0, 1];
-  /// along Béziers they may have other points. Throws FileError.
+  /// The curves of a file that patched() wrote, Béziers flattened as here, or to within this part of that tolerance,
+  /// (0, 1]; there they may have other points. Throws FileError.
   std::vector<Curve> read_back(const std::string& bytes, double part_of_tolerance = 1) const;
 
  private:
@@ -166,8 +166,9 @@ class CurveDocument {
 /// not hold; empty: all holds. Throws FileError.
 std::string curve_file_faults(const CurveDocument& document, const std::string& bytes, const CurveResult& result);
 
-/// The bytes of a file for a result, by patched(): as many curves as the certificate allows are written smoothly, and
-/// all digits only where it asks for them. curve_file_faults() says whether it holds then. Throws FileError.
+/// The bytes of a file for a result, by patched(): as many curves are written smoothly, and as few digits, as the
+/// certificate allows, and as do not cross either where they are cut sixteen times as finely. curve_file_faults() says
+/// whether the certificate holds then. Throws FileError.
 std::string written_curves(const CurveDocument& document, const CurveResult& result);
 
 /// The integrand of the Gaussian self-contact energy over pairs of points of one curve (paper eq. (1), Fig. 4), with

@@ -111,7 +111,8 @@ struct KnotTube {
   double radius = 0;  ///< 0: none was found, and there is no surface
 };
 /// The thickest of some radii, from 0.02 of the diagonal of the link down to 5e-6 of it, for which is_clear_tube holds.
-/// spanning: a surface of triangles that spans the link. Throws std::invalid_argument as check_link does.
+/// spanning: a surface of triangles that spans the link. Throws std::invalid_argument as spanning_boundary and
+/// check_link do.
 KnotTube knot_tube(const Link& link, const SurfaceView& spanning);
 /// Whether a tube is closed, does not run through itself, and each of its components meets the surface in one connected
 /// set of pairs of faces; contacts in neighbouring faces count as one. By exact arithmetic. Both surfaces are of

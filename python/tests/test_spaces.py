@@ -59,6 +59,8 @@ def test_a_relaxed_wire_is_spanned_and_shown_by_a_tube():
     assert tube.radius * 0.99 < distances.min() and distances.max() < 2 * tube.radius
     # Where the surface's own corners are elsewhere, a tube around the link does not meet it: there is none.
     assert unsnarl.knot_tube(wire.points, surface.positions + 100, surface.faces).radius == 0
+    with pytest.raises(ValueError, match="a triangle mesh is due"):
+        unsnarl.knot_tube(wire.points, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
     assert unsnarl.relaxed_wire(knot, time_limit=1e-9).status == "time_limit"
     with pytest.raises(ValueError, match="component"):
         unsnarl.relaxed_wire(unsnarl.knot_of_table("hopf"))

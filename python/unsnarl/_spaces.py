@@ -157,8 +157,8 @@ class RelaxedWire:
 def relaxed_wire(knot: Any, *, time_limit: float = 0, progress: OnProgress = None) -> RelaxedWire:
     """Lets a knot repel itself until it comes to rest. Every step is proven to be an isotopy; its length stays.
 
-    Takes an array (n, 3) of at most 2,000 points, or a list of one, the seconds after which to stop (0: none), and
-    progress as seifert_surface does. Raises ValueError for what is no knot.
+    knot: an array (n, 3) of at most 2,000 points, or a list of one. time_limit: seconds after which to stop; 0: none.
+    progress: as in seifert_surface. Raises ValueError for what is no knot.
     """
     polygon = polylines_of(knot, 3, "component")
     made = call_and_wait("relaxed_wire", polygon.struct(), options_of(time_limit=time_limit), progress=progress)

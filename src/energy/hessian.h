@@ -68,7 +68,8 @@ class Hessian {
   void apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const;
   /// Inverses of the 3 x 3 blocks on the diagonal.
   void inverse_blocks(std::vector<Eigen::Matrix3d>& blocks) const;
-  /// Its lower triangle as a matrix, three rows an unknown.
+  /// Its lower triangle as a matrix, three rows an unknown. A dense term makes as many blocks as it has pairs of
+  /// unknowns.
   Eigen::SparseMatrix<double> lower_triangle() const;
 
  private:

@@ -37,16 +37,14 @@ Search search_line(NewtonProblem& problem, const NewtonOptions& options, const E
   return Search::none;
 }
 
-/// The Newton step; zero where the Hessian has no factor.
-void solve_by_factor(const Eigen::SparseMatrix<double>& lower_triangle, const Eigen::Matrix3Xd& gradient,
-                     Eigen::Matrix3Xd& step) {
+/// The Newton step. False: the matrix is not positive definite as it is rounded, and there is no step.
+bool solve_directly(const Eigen::SparseMatrix<double>& lower_triangle, const Eigen::Matrix3Xd& gradient,
+                    Eigen::Matrix3Xd& step) {
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(lower_triangle);
+  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0)) return false;
   fit(step, 3, static_cast<Index>(gradient.cols()));
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(lower_triangle);
-  if (factor.info() == Eigen::Success) {
-    step.reshaped() = -factor.solve(gradient.reshaped());
-  } else {
-    step.setZero();
-  }
+  step.reshaped() = -factors.solve(gradient.reshaped());
+  return true;
 }
 
 /// Whether the last steps lowered the value by less than the wanted share. `falls`: of all steps; `value`: now.
@@ -69,9 +67,7 @@ NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& option
   double value = problem.linearise(gradient);
   while (result.iterations < options.max_steps) {
     if (stop && (result.stopped = stop())) break;
-    if (options.factors) {
-      solve_by_factor(problem.lower_triangle(), gradient, step);
-    } else {
+    if (!options.direct_solver || !solve_directly(problem.lower_triangle(), gradient, step)) {
       problem.inverse_blocks(blocks);
       result.solver_iterations += pcg.solve([&](const auto& v, auto& out) { problem.apply_hessian(v, out); }, blocks,
                                             -gradient, step, options.solver);

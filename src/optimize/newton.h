@@ -44,7 +44,9 @@ struct NewtonOptions {
   double sufficient_decrease = 1e-4;
   int max_halvings = 40;  ///< The line search halves a step this many times at most (unit: halvings)
   PcgOptions solver;
-  bool factors = false;  ///< steps are solved by a sparse factor of the Hessian, not by conjugate gradients
+  /// Steps are solved by a sparse LDL^T factorisation, and by conjugate gradients where the Hessian, as it is rounded,
+  /// is not positive definite.
+  bool direct_solver = false;
   /// Ends when in `window` steps the value fell by less than this share of what it was at the start, without what
   /// unknowns that do not move any more have in it (no unit)
   double decrease = 0;
@@ -58,9 +60,9 @@ struct NewtonResult {
   bool stopped = false;  ///< by the caller
 };
 
-/// Minimises from the current point of the problem: Newton steps by preconditioned conjugate gradients or by a factor,
-/// each shortened by limit(), then by halving until the filtered step satisfies Armijo's condition. Never accepts a
-/// point with a larger value than the one before. `stop` is asked once a step.
+/// Minimises from the current point of the problem: Newton steps by preconditioned conjugate gradients or a direct
+/// solver, each shortened by limit(), then by halving until the filtered step satisfies Armijo's condition. Never
+/// accepts a point with a larger value than the one before. `stop` is asked once a step.
 NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& options,
                              const std::function<bool()>& stop = {});
 

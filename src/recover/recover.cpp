@@ -175,7 +175,7 @@ int Recovery::step(const std::vector<std::uint8_t>& moves, double activation, in
   if (!problem_.start(moves, activation, newton.motion, options_.stationary_steps)) return 0;
   newton.max_steps = most;
   newton.solver = options_.solver;
-  newton.factors = options_.factors;
+  newton.direct_solver = options_.direct_solver;
   newton.decrease = decrease;
   newton.window = options_.stop_window;
   int taken = result_.iterations;
@@ -294,7 +294,8 @@ RecoverOptions RecoverOptions::paper() {
   options.stop_window = 1;
   options.stationary_steps = std::numeric_limits<int>::max();
   options.stop_activation = 0.01;
-  options.factors = true;
+  options.solver = {1e-6, 2000};
+  options.direct_solver = true;
   options.step.shorten_all = true;
   options.step.kept_distance = CcdOptions{}.slack;
   options.objective.time_step = 1;

@@ -106,11 +106,11 @@ struct RecoverOptions {
   int stationary_steps = 2;
   /// Solver of the Newton steps: relative tolerance of the preconditioned residual (no unit)
   PcgOptions solver = {0.1};
-  bool factors = false;  ///< Newton steps are solved by a sparse factor of the Hessian, not by conjugate gradients
+  bool direct_solver = false;  ///< Newton steps are solved as NewtonOptions::direct_solver says
 
   /// The recovery of Minarčík, Liu, Crane, Li: Untangling Surfaces via Shape and Mesh Repulsion, §3.5.1: up to 500
-  /// Newton steps with artificial time steps (the paper names no size; 1 weighs as much as the pull), each solved by a
-  /// factor in place of the paper's conjugate gradients to 1e-6 [E272], one activation distance, no active region,
+  /// Newton steps with artificial time steps (the paper names no size; 1 weighs as much as the pull), each solved
+  /// directly in place of the paper's conjugate gradients to 1e-6 [E272], one activation distance, no active region,
   /// nothing against flipped faces or for volumes, no cap of a step but collisions; ends early only where no step
   /// lowers the energy any more or a Newton step moves no vertex by a hundredth of the activation distance [E271].
   static RecoverOptions paper();

@@ -10,8 +10,9 @@
 namespace unsnarl {
 namespace {
 
-/// Bends are looked at again whenever this part of a curve's own crossings is opened [E274] (unit: crossings)
-constexpr double part_a_look = 0.125;
+/// Of a curve's own crossings this part is opened in the order of their bends; then bends are sorted again [E274]
+/// (unit: crossings)
+constexpr double opened_a_sort = 0.125;
 
 /// The waypoints of a curve between two of its crossings, or between a crossing and an end of the curve: from behind
 /// `from` until before `to`, around the end of a closed curve.
@@ -32,13 +33,14 @@ class Rerouting {
       : curves_(curves), stop_(stop), ways_(curves.ways) {}
 
   ReroutedCurves operator()() {
-    for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) turn_all_loops(c);
+    for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) turn_all_loops(c, stop_);
     while (!stop_()) {  // else curves may still cross themselves
-      const std::optional<Exchange> next = shortest_exchange();
+      std::optional<Exchange> next = shortest_exchange(true);
+      if (!next) next = shortest_exchange(false);
       if (!next) break;
       exchange(*next);
-      turn_all_loops(next->a.chain);
-      turn_all_loops(next->b.chain);
+      // No curve is left that crosses itself because of the exchange.
+      for (const Index c : {next->a.chain, next->b.chain}) turn_all_loops(c, [] { return false; });
     }
     for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c)
       if (is_closed(c)) renumber(c);
@@ -74,7 +76,7 @@ class Rerouting {
   }
 
   /// Turns loops of a curve until it does not cross itself, first where the strands go on the straightest.
-  void turn_all_loops(Index chain) {
+  void turn_all_loops(Index chain, const std::function<bool()>& stop) {
     const Way way = ways_[chain];
     std::vector<std::pair<Index, Index>> visits;  // of crossings that the curve passes twice
     std::vector<Index> first(curves_.crossings.size(), -1);
@@ -91,14 +93,14 @@ class Rerouting {
       const double straight = direction(way[visit.first]).dot(direction(way[visit.second]));
       return sequence.is_backwards(visit.first) == sequence.is_backwards(visit.second) ? straight : -straight;
     };
-    while (!visits.empty() && !stop_()) {
-      // Each turn changes the sign of the bend of many; those that are worse now wait for the next look.
+    while (!visits.empty() && !stop()) {
+      // Each turn changes the sign of the bend of many; those that are worse now wait for the next sort.
       std::vector<std::pair<double, std::size_t>> by_bend;
       for (std::size_t k = 0; k < visits.size(); ++k) by_bend.emplace_back(bend(visits[k]), k);
       std::sort(by_bend.begin(), by_bend.end());
-      auto wanted = static_cast<Index>(part_a_look * static_cast<double>(visits.size())) + 1;
+      auto wanted = static_cast<Index>(opened_a_sort * static_cast<double>(visits.size())) + 1;
       for (const auto& [then, k] : by_bend) {
-        if (wanted == 0 || stop_()) break;
+        if (wanted == 0 || stop()) break;
         if (bend(visits[k]) > then) continue;
         const Index one = sequence.position_of(visits[k].first), other = sequence.position_of(visits[k].second);
         sequence.reverse(std::min(one, other) + 1, std::abs(one - other) - 1);
@@ -165,24 +167,30 @@ class Rerouting {
     const Arc one = arc_between(m, chain, p, q), other = arc_between(m, chain, q, p);
     return other.length < one.length ? other : one;
   }
+  /// This arc of a closed curve, or the rest of the curve: the one in which a place lies.
+  Arc arc_with(const Measures& m, const Arc& arc, Index place) const {
+    const auto size = static_cast<Index>(ways_[arc.chain].size());
+    const auto ahead = [&](Index k) { return (k - arc.from + size) % size; };
+    return ahead(place) < ahead(arc.to) ? arc : arc_between(m, arc.chain, arc.to, arc.from);
+  }
   Arc shorter_tail(const Measures& m, Index chain, Index p) const {
     const Arc one = arc_between(m, chain, -1, p);
     const Arc other = arc_between(m, chain, p, static_cast<Index>(ways_[chain].size()));
     return other.length < one.length ? other : one;
   }
 
-  /// Of an open curve and a closed one that cross an odd number of times one crossing stays, whatever is exchanged: the
-  /// one that is nearest to an end of the open curve, which is to be drawn back behind it. One flag a crossing.
-  std::vector<std::uint8_t> crossings_left(const std::vector<Measures>& measures) const {
+  /// Of each open curve and closed one that cross an odd number of times the crossing that is nearest to an end of the
+  /// open curve.
+  std::map<std::pair<Index, Index>, Index> odd_crossings(const std::vector<Measures>& measures) const {
     std::vector<Index> closed_curve(curves_.crossings.size(), -1);
     for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c)
       for (const Waypoint& point : ways_[c])
         if (is_closed(c) && point.is_crossing()) closed_curve[point.crossing] = c;
-    std::vector<std::uint8_t> is_left(curves_.crossings.size(), 0);
     struct Met {
       Index count = 0, nearest = -1;
       double length = std::numeric_limits<double>::infinity();
     };
+    std::map<std::pair<Index, Index>, Index> odd;
     for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) {
       if (is_closed(c)) continue;
       std::map<Index, Met> met;  // of each closed curve
@@ -197,13 +205,16 @@ class Rerouting {
         with.nearest = point.crossing;
       }
       for (const auto& [other, with] : met)
-        if (with.count % 2 == 1 && with.nearest >= 0) is_left[with.nearest] = 1;
+        if (with.count % 2 == 1 && with.nearest >= 0) odd[{c, other}] = with.nearest;
     }
-    return is_left;
+    return odd;
   }
 
   /// The exchange of the shortest parts; none: nothing can be exchanged.
-  std::optional<Exchange> shortest_exchange() const {
+  /// all_open: of an open curve and a closed one that cross an odd number of times, the open one takes the part of the
+  /// other in which the odd crossing lies, so that it crosses itself there, which is opened by turning the loop.
+  /// Otherwise one crossing stays of such a pair.
+  std::optional<Exchange> shortest_exchange(bool all_open) const {
     std::vector<Measures> measures;
     // Where each crossing is passed: by two curves, since no curve crosses itself.
     std::vector<std::array<std::pair<Index, Index>, 2>> places(curves_.crossings.size());
@@ -212,7 +223,12 @@ class Rerouting {
       for (Index k = 0; k < static_cast<Index>(ways_[c].size()); ++k)
         if (ways_[c][k].is_crossing()) places[ways_[c][k].crossing][ways_[c][k].strand] = {c, k};
     }
-    const std::vector<std::uint8_t> is_left = crossings_left(measures);
+    std::map<std::pair<Index, Index>, Index> odd;
+    if (all_open) odd = odd_crossings(measures);
+    const auto odd_crossing = [&](Index c, Index other) {
+      const auto found = odd.find(is_closed(c) ? std::pair{other, c} : std::pair{c, other});
+      return found == odd.end() ? -1 : found->second;
+    };
     std::optional<Exchange> best;
     const auto offer = [&](const Exchange& exchange) {
       if (!(exchange.cost() < (best ? best->cost() : std::numeric_limits<double>::infinity()))) return;
@@ -228,6 +244,11 @@ class Rerouting {
       const auto [other, p_there] = places[from.crossing][1 - from.strand];
       const Index q_there = places[to.crossing][1 - to.strand].second;
       Exchange exchange{shorter_arc(measures[c], c, p, q), shorter_arc(measures[other], other, p_there, q_there)};
+      if (const Index x = odd_crossing(c, other); x >= 0) {
+        Arc& of_closed = is_closed(c) ? exchange.a : exchange.b;
+        const auto [one, there] = places[x][0].first == of_closed.chain ? places[x][0] : places[x][1];
+        of_closed = arc_with(measures[one], of_closed, there);
+      }
       exchange.same_direction = (exchange.a.from == p) == (exchange.b.from == p_there);
       offer(exchange);
     };
@@ -235,8 +256,9 @@ class Rerouting {
       std::map<Index, std::pair<Index, Index>> seen;  // of each other curve, its first and last crossing so far
       for (Index k = 0; k < static_cast<Index>(ways_[c].size()); ++k) {
         const Waypoint& point = ways_[c][k];
-        if (!point.is_crossing() || is_left[point.crossing] != 0) continue;
+        if (!point.is_crossing()) continue;
         const auto [other, there] = places[point.crossing][1 - point.strand];
+        if (odd_crossing(c, other) == point.crossing) continue;
         if (const auto [entry, is_first] = seen.emplace(other, std::pair{k, k}); !is_first) {
           offer_arcs(c, entry->second.second, k);
           entry->second.second = k;

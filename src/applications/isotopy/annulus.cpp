@@ -22,6 +22,7 @@ constexpr int annulus_iterations = 30;  ///< Iterations with each range, at most
 constexpr int annulus_look_every = 5;
 /// After this many iterations untangling ends unless tangles have become fewer by the share below (unit: iterations)
 constexpr int annulus_trial = 10;
+static_assert(annulus_trial % annulus_look_every == 0, "tangles are counted when the trial ends");
 /// Of the tangles that are there at first, at most so many may be left after the trial [E275] (no unit)
 constexpr double annulus_trial_left = 0.8;
 

@@ -7,6 +7,7 @@
 
 #include "applications/isotopy/circles.h"
 #include "applications/isotopy/corner_removal.h"
+#include "applications/isotopy/general_position.h"
 #include "geometry/portable_math.h"
 #include "geometry/predicates.h"
 
@@ -47,6 +48,8 @@ class Shrinking {
   }
 
   TrianglesWay run() {
+    add_ring();
+    c_.x = in_general_position(c_, stop_);
     add_ring();
     while (!stop_()) {
       remove_all();

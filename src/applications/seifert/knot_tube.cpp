@@ -73,6 +73,7 @@ bool is_clear_tube(const SurfaceView& tube, const SurfaceView& spanning) {
 
 KnotTube knot_tube(const Link& link, const SurfaceView& spanning) {
   check_link(link);
+  spanning_boundary(spanning);
   Box box;
   for (const std::vector<double>& p : link.components)
     for (std::size_t k = 0; k < p.size(); k += 3) box.extend(Vec3(p[k], p[k + 1], p[k + 2]));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 
@@ -184,8 +185,11 @@ TEST(CurveFileFaults, random_beziers_are_written_as_beziers_that_do_not_cross) {
     ASSERT_EQ(result.status, Status::embedded) << seed;
     const std::string bytes = written_curves(document, result);
     EXPECT_EQ(curve_file_faults(document, bytes, result), "") << seed;
-    const std::vector<Curve> written = document.read_back(bytes);
+    const std::vector<Curve> written = document.read_back(bytes), finer = document.read_back(bytes, 0.1);
     EXPECT_EQ(oracle::count_crossings(written, {}), 0U) << seed;
+    for (std::size_t c = 0; c < written.size(); ++c)
+      if (written[c].tolerance > 0) EXPECT_GT(finer[c].size(), written[c].size()) << seed;
+    for (const double part : {0.0, 1.1}) EXPECT_THROW(document.read_back(bytes, part), std::invalid_argument);
     ASSERT_EQ(flattened(bytes).size(), written.size());
     EXPECT_EQ(oracle::count_crossings(flattened(bytes), {}), 0U) << seed;
     for (const Curve& curve : written) {
