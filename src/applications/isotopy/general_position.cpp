@@ -8,7 +8,7 @@
 namespace unsnarl {
 namespace {
 
-/// How far a corner moves along each axis, at most (unit: distance of its edges to what they do not touch)
+/// How far a corner moves along each axis, at most [E281] (unit: distance of its edges to what they do not touch)
 constexpr double shaken_by = 0.014;
 
 /// Of each corner, the distance to the nearest edge that does not touch the edge after it; of neighbouring edges, that
