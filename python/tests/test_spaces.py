@@ -57,7 +57,7 @@ def test_a_relaxed_wire_is_spanned_and_shown_by_a_tube():
     assert tube.radius > 0 and len(unsnarl.find_intersections(tube.positions, tube.faces)) == 0
     distances = np.linalg.norm(tube.positions[:, None] - wire.points[None], axis=2).min(axis=1)
     assert tube.radius * 0.99 < distances.min() and distances.max() < 2 * tube.radius
-    # Where the surface's own corners are elsewhere, a tube around the link does not meet it: there is none.
+    # A tube has to meet the surface. One that is far away is not met, so there is no tube.
     assert unsnarl.knot_tube(wire.points, surface.positions + 100, surface.faces).radius == 0
     with pytest.raises(ValueError, match="a triangle mesh is due"):
         unsnarl.knot_tube(wire.points, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])

@@ -90,7 +90,7 @@ TEST(RerouteCrossings, a_line_that_ends_within_a_curve_takes_the_part_of_it_with
     return find_meetings(after.net, before.x).size();
   };
   for (const double end : {-1.0, 9.0}) EXPECT_EQ(left_of(end), 0U) << end;
-  // Where that part has a fixed corner, two crossings are opened, and one stays.
+  // A part with a fixed corner is not exchanged: two crossings are opened, and one stays.
   letter.fixed = {0, 1, 0, 0, 0, 0, 0, 0};
   EXPECT_EQ(left_of(-1), 1U);
 }

@@ -10,8 +10,8 @@
 namespace unsnarl {
 namespace {
 
-/// Of a curve's own crossings this part is opened in the order of their bends; then bends are sorted again [E274]
-/// (unit: crossings)
+/// A curve's own crossings are sorted by their bends, and this part of them is opened before they are sorted again
+/// [E274] (unit: crossings of the curve)
 constexpr double opened_a_sort = 0.125;
 
 /// The waypoints of a curve between two of its crossings, or between a crossing and an end of the curve: from behind
@@ -34,7 +34,7 @@ class Rerouting {
 
   ReroutedCurves operator()() {
     for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) turn_all_loops(c, stop_);
-    while (!stop_()) {  // else curves may still cross themselves
+    while (!stop_()) {  // once stopped, curves may still cross themselves, and nothing can be exchanged
       std::optional<Exchange> next = shortest_exchange(true);
       if (!next) next = shortest_exchange(false);
       if (!next) break;
@@ -179,8 +179,8 @@ class Rerouting {
     return other.length < one.length ? other : one;
   }
 
-  /// Of each open curve and closed one that cross an odd number of times the crossing that is nearest to an end of the
-  /// open curve.
+  /// The crossing that is nearest to an end of the open curve, for each pair of an open and a closed curve that cross
+  /// an odd number of times. The key is (open, closed).
   std::map<std::pair<Index, Index>, Index> odd_crossings(const std::vector<Measures>& measures) const {
     std::vector<Index> closed_curve(curves_.crossings.size(), -1);
     for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c)
@@ -211,9 +211,8 @@ class Rerouting {
   }
 
   /// The exchange of the shortest parts; none: nothing can be exchanged.
-  /// all_open: of an open curve and a closed one that cross an odd number of times, the open one takes the part of the
-  /// other in which the odd crossing lies, so that it crosses itself there, which is opened by turning the loop.
-  /// Otherwise one crossing stays of such a pair.
+  /// all_open: an open curve takes that part of a closed one in which their odd crossing lies. It then crosses itself
+  /// there, and turning the loop opens this crossing too. Otherwise such a pair keeps one crossing.
   std::optional<Exchange> shortest_exchange(bool all_open) const {
     std::vector<Measures> measures;
     // Where each crossing is passed: by two curves, since no curve crosses itself.

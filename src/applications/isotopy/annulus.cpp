@@ -20,10 +20,10 @@ constexpr std::array<double, 3> annulus_ranges = {8, 4, 2};
 constexpr int annulus_iterations = 30;  ///< Iterations with each range, at most (unit: iterations)
 /// Intersections are counted after this many iterations (unit: iterations)
 constexpr int annulus_look_every = 5;
-/// After this many iterations untangling ends unless tangles have become fewer by the share below (unit: iterations)
+/// Untangling ends after this many iterations if more than the share below of the tangles is left (unit: iterations)
 constexpr int annulus_trial = 10;
 static_assert(annulus_trial % annulus_look_every == 0, "tangles are counted when the trial ends");
-/// Of the tangles that are there at first, at most so many may be left after the trial [E275] (no unit)
+/// Share of the tangles at the start that may be left after the trial [E275] (no unit)
 constexpr double annulus_trial_left = 0.8;
 
 double perimeter(const Points2& p) {

@@ -11,8 +11,8 @@ namespace {
 /// How far a corner moves along each axis, at most [E281] (unit: distance of its edges to what they do not touch)
 constexpr double shaken_by = 0.014;
 
-/// Of each corner, the distance to the nearest edge that does not touch the edge after it; of neighbouring edges, that
-/// of the end of one to the other.
+/// The room of the edge after each corner: its distance to the nearest edge that does not touch it, and the distances
+/// of the far ends of neighbouring edges to it, and of its own ends to them.
 std::vector<double> room_of_edges(const Corners& c, const std::function<bool()>& stop) {
   const auto n = static_cast<Index>(c.x.cols());
   std::vector<double> room(n, std::numeric_limits<double>::infinity());

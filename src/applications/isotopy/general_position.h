@@ -6,10 +6,11 @@
 
 namespace unsnarl {
 
-/// Places near those of simple, disjoint polygons, of which no three are in line but by chance: corners of drawings
-/// often are, and removals would then lead edges past corners at a distance of rounding. Every corner goes a random
-/// way, at most a fiftieth of the distance of its edges to what they do not touch, so that the polygons stay simple and
-/// disjoint if corners go straight there. All points are corners. The points as they are where stop() says true.
+/// Places near the corners of simple, disjoint polygons, in general position: drawings often have corners in line, and
+/// removals would then lead edges past corners at a distance of rounding. Every corner goes a random way of at most a
+/// fiftieth of the distance from its edges to what these do not touch. The polygons stay simple and disjoint while
+/// corners go straight to their places. Precondition: all points are corners. If stop() says true, the points are
+/// returned as they are.
 Points2 in_general_position(const Corners& corners, const std::function<bool()>& stop);
 
 }  // namespace unsnarl

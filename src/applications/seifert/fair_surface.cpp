@@ -81,7 +81,8 @@ struct Bends {
   double count = 0;  ///< edges
 };
 
-/// Of all edges inside the surface that end at the vertex or lie opposite to it, those at the boundary's vertices too.
+/// Sums the bends at all edges inside the surface that end at the vertex or lie opposite to it. Edges that end at the
+/// boundary's vertices are among them.
 Bends bends_around(const EmbeddedMesh& mesh, Index v) {
   Bends bends;
   const Vec3 p = mesh.position(v);

@@ -58,8 +58,7 @@ std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const 
 /// Room for windings of the surface around an edge, at the narrowest crossing: width times length, an area.
 double narrowest_nesting(const LinkDiagram& diagram);
 
-/// Of this view and some near it that are as simple, the one with largest narrowest_nesting(): views are turned by
-/// smaller and smaller angles.
+/// Turns a view by smaller and smaller angles, as long as it stays as simple, toward the largest narrowest_nesting().
 LinkDiagram roomier_diagram(const Link& link, LinkDiagram diagram, const std::function<bool()>& stop = {});
 
 /// The Alexander polynomial, all variables equal, by Fox calculus on the Wirtinger presentation; without units.

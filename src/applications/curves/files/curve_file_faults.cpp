@@ -19,8 +19,8 @@ constexpr double joint_apart_rel = 1e-8;
 /// from them, and both are flattened (unit: tolerances of flattening)
 constexpr double most_apart = 10;
 
-/// Béziers that are nearer to each other than their polylines may cross where these don't. So curves are chosen to be
-/// written as Béziers by polylines this much nearer to them (unit: tolerances of flattening)
+/// Béziers may cross where their polylines do not. So curves are written as Béziers only if polylines within this part
+/// of the tolerance do not cross either (unit: tolerances of flattening)
 constexpr double chosen_part_of_tolerance = 1.0 / 16;
 
 /// Rounds in which curves at fault are written more plainly, before all are (unit: rounds)
@@ -131,7 +131,7 @@ std::string written_curves(const CurveDocument& document, const CurveResult& res
         is_another = true;
       }
       if (is_another) continue;
-      if (is_certified) return bytes;  // where it crosses, no curve can be written more plainly
+      if (is_certified) return bytes;  // the finer polylines cross where both curves are polylines already
       break;
     }
   }

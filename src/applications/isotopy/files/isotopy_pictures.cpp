@@ -120,7 +120,7 @@ std::string isotopy_frame_svg(const Isotopy& isotopy, double time) {
 
 std::string isotopy_animation_svg(const Isotopy& isotopy, int frames) {
   if (frames < 2 || frames > 1000) throw std::invalid_argument(fmt::format("frames is {}; give 2 to 1000", frames));
-  // Where corners are removed drawings have their own numbers of points, so one replaces the other.
+  // Removing corners changes the number of points from drawing to drawing, and browsers cannot interpolate these.
   const bool is_smooth = isotopy.method != IsotopyMethod::shortening && isotopy.rings.size() >= 4;
   std::vector<std::vector<Curve>> drawings;
   if (is_smooth)
