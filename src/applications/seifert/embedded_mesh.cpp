@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "contact/distances.h"
 #include "geometry/portable_math.h"
@@ -15,6 +16,8 @@ namespace {
 /// The gap that is asked of two triangles, at most, since those of one sheet are near each other (unit: their shortest
 /// edge)
 constexpr double gap_of_edge = 0.3;
+/// Faces of a needle that is cut off, at most (unit: faces)
+constexpr std::size_t most_faces_cut_off = 300;
 /// A fold is sharp where one plus the inner product of the normals is below this, 20 degrees between the faces (no
 /// unit)
 constexpr double sharp_fold = 0.06;
@@ -370,6 +373,53 @@ bool EmbeddedMesh::flip(const Edge& edge) {
   if (!is_improved(was, faces, old, a, x_[a])) return false;
   replace(old, faces);
   return true;
+}
+
+bool EmbeddedMesh::cut_off(const Edge& edge) {
+  const std::array<Index, 2> beside = faces_at(edge);
+  if (beside[1] < 0) return false;
+  const std::vector<Index> of_a = neighbours(edge[0]), of_b = neighbours(edge[1]);
+  std::vector<Index> common;
+  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
+  for (const Index c : common) {
+    if (place_of(faces_[beside[0]], c) >= 0 || place_of(faces_[beside[1]], c) >= 0) continue;
+    for (const Index first : beside) {
+      const std::vector<Index> disc = disc_within({edge[0], edge[1], c}, first);
+      if (disc.empty()) continue;
+      // The triangle runs along the edge as the face beside it that goes.
+      const Triangle& t = faces_[first];
+      const bool is_forward = t[(place_of(t, edge[0]) + 1) % 3] == edge[1];
+      const std::array<Triangle, 1> lid{is_forward ? Triangle{edge[0], edge[1], c} : Triangle{edge[1], edge[0], c}};
+      std::vector<Triangle> before;
+      for (const Index f : disc) before.push_back(faces_[f]);
+      if (!is_improved(before, lid, disc, edge[0], x_[edge[0]])) continue;
+      replace(disc, lid);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<Index> EmbeddedMesh::disc_within(const Triangle& around, Index first) const {
+  std::vector<Index> faces{first};
+  std::set<Index> seen{first}, vertices;
+  std::set<Edge> edges;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const Triangle& t = faces_[faces[k]];
+    for (int i = 0; i < 3; ++i) {
+      const Edge edge{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])};
+      vertices.insert(t[i]);
+      edges.insert(edge);
+      if (place_of(around, edge[0]) >= 0 && place_of(around, edge[1]) >= 0) continue;
+      const std::array<Index, 2> beside = faces_at(edge);
+      if (beside[1] < 0) return {};
+      for (const Index f : beside)
+        if (seen.insert(f).second) faces.push_back(f);
+    }
+    if (faces.size() > most_faces_cut_off) return {};
+  }
+  const auto euler = static_cast<Index>(vertices.size() + faces.size()) - static_cast<Index>(edges.size());
+  return euler == 1 ? faces : std::vector<Index>{};
 }
 
 SpanningMesh EmbeddedMesh::compact() const {

@@ -82,12 +82,17 @@ class EmbeddedMesh {
   bool split(const Edge& edge);
   bool collapse(const Edge& edge, double longest);
   bool flip(const Edge& edge);
+  /// Replaces a disc inside the surface by one triangle, where three edges around it, this one among them, are no face:
+  /// a needle is cut off at its foot. collapse() cannot do it, since the surface would touch itself.
+  bool cut_off(const Edge& edge);
 
   /// Without what was removed.
   SpanningMesh compact() const;
 
  private:
   std::vector<Index> neighbours(Index v) const;
+  /// The faces on the side of `first` of three edges, without an end of the surface; empty: they are no disc, or many.
+  std::vector<Index> disc_within(const Triangle& around, Index first) const;
   Vec3 normal(const Triangle& t) const;  // not of unit length
   /// How far the thinnest of the faces is from being too thin: 0: no area; 1: none is thin.
   double shape(std::span<const Triangle> faces) const;
