@@ -50,7 +50,7 @@ void collapse_short_edges(EmbeddedMesh& mesh, double edge, Pace& pace) {
   for (const Edge& e : mesh.interior_edges()) {
     if (!pace()) return;
     if (!mesh.is_alive(e[0]) || !mesh.is_alive(e[1]) || length(mesh, e) > collapse_below * edge) continue;
-    if (!mesh.collapse(e, split_above * edge)) mesh.cut_off(e);
+    if (!mesh.collapse(e, split_above * edge)) mesh.cut_off(e);  // [E282]
   }
 }
 
